@@ -29,7 +29,7 @@ pub use self::answer::{FigureSlopes, Sensitivity, SensitivityQuestion};
 use self::instants::{Derived, derived};
 pub(crate) use self::quantity::Quantity;
 use self::quantity::solved;
-use self::rivals::rival;
+use self::rivals::{plateau, rival};
 pub use self::tolerance::{APART, KeyTolerance, LinearLimit, ToleranceStack, stacks};
 
 /// The exact derivatives of the figures of a scenario.
@@ -57,16 +57,19 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
     let mut sampled = Vec::with_capacity(claims.len());
     for (figure, claim) in question.figures.iter().zip(&claims) {
         let values = scenario::sampled_values(claim, &run)?;
-        sampled.push((figure.of(&run, &values)?, values));
+        let found = figure.of(&run, &values)?;
+        let tied = found.rows.iter().map(|row| plateau(*row, &values, &run)).collect();
+        sampled.push(Sampled { found, tied, values });
     }
     let rows = rows(&sampled, case.grid.len());
     let derived = derived(case, slopes, &chosen, &claims, &rows, by_input)?;
     let keys: Vec<CaseKey> = chosen.iter().map(|key| slopes.keys[*key].clone()).collect();
     let mut figures = Vec::with_capacity(sampled.len());
-    for (index, (found, values)) in sampled.into_iter().enumerate() {
+    for (index, own) in sampled.into_iter().enumerate() {
         let figure = &question.figures[index];
-        check_agreement(figure, &found, &values, index, &derived)?;
-        let by = figure_slopes(figure, &found, &values, index, &derived, keys.len());
+        check_agreement(figure, &own.found, &own.values, index, &derived)?;
+        let by = figure_slopes(figure, &own, index, &derived, &keys);
+        let Sampled { found, values, .. } = own;
         let has_kink = by.iter().any(|own| own.is_nan());
         figures.push(FigureSlopes {
             figure: figure.clone(),
@@ -133,13 +136,21 @@ fn claim(figure: &TurnFigure, case: &Case) -> Result<Claim> {
     Ok(claim)
 }
 
+/// A figure with the values of its quantity in all rows.
+struct Sampled {
+    found: SampledFigure,
+    /// For each row of `found`: the successive instants with the same value.
+    tied: Vec<Vec<usize>>,
+    values: Vec<f64>,
+}
+
 /// The rows that determine the figures, in ascending order. If any figure is a mean or a root mean square, every row
 /// is returned.
-fn rows(sampled: &[(SampledFigure, Vec<f64>)], count: usize) -> Vec<usize> {
-    if sampled.iter().any(|(found, _)| found.rows.is_empty()) {
+fn rows(sampled: &[Sampled], count: usize) -> Vec<usize> {
+    if sampled.iter().any(|own| own.found.rows.is_empty()) {
         return (0..count).collect();
     }
-    let mut rows: Vec<usize> = sampled.iter().flat_map(|(found, _)| found.rows.iter().copied()).collect();
+    let mut rows: Vec<usize> = sampled.iter().flat_map(|own| own.tied.iter().flatten().copied()).collect();
     rows.sort_unstable();
     rows.dedup();
     rows
@@ -176,18 +187,33 @@ fn check_agreement(
 /// Computes the derivatives of a figure from the derivatives of its quantity.
 fn figure_slopes(
     figure: &TurnFigure,
-    found: &SampledFigure,
-    values: &[f64],
+    sampled: &Sampled,
     index: usize,
     derived: &Derived,
-    keys: usize,
+    keys: &[CaseKey],
 ) -> Vec<f64> {
+    let Sampled { found, tied, values } = sampled;
     let at = |row: usize, key: usize| derived.at(index, row).slopes[key];
+    // The effect of a change of a key by its value; by one unit if the value is zero.
+    let weight = |key: usize| if keys[key].value == 0.0 { 1.0 } else { keys[key].value.abs() };
+    let largest = |rows: &[usize], of: &dyn Fn(usize) -> f64| {
+        rows.iter().fold(0.0, |most: f64, row| most.larger_number(of(*row).abs()))
+    };
+    let effect = (0..keys.len()).map(|key| weight(key) * largest(&tied.concat(), &|row| at(row, key)));
+    let effect = effect.fold(found.value.abs(), f64::larger);
+    // The derivative at the extreme number `place`; NaN if the derivatives at equal successive instants differ.
+    let extreme = |place: usize, key: usize| {
+        let (rows, own) = (&tied[place], at(found.rows[place], key));
+        let apart = largest(rows, &|row| at(row, key) - own);
+        let allowed = (AGREEMENT * largest(rows, &|row| at(row, key))).larger(ROUNDING * effect / weight(key));
+        if apart <= allowed { own } else { f64::NAN }
+    };
     let one = |key: usize| match (figure.statistic, found.rows.as_slice()) {
         (Statistic::MaxAbs, [row]) if values[*row] == 0.0 => f64::NAN,
-        (Statistic::MaxAbs, [row]) => values[*row].signum() * at(*row, key),
-        (Statistic::Range, [most, least]) => at(*most, key) - at(*least, key),
-        (Statistic::Max | Statistic::Min | Statistic::At(_), [row]) => at(*row, key),
+        (Statistic::MaxAbs, [row]) => values[*row].signum() * extreme(0, key),
+        (Statistic::Range, [_, _]) => extreme(0, key) - extreme(1, key),
+        (Statistic::Max | Statistic::Min, [_]) => extreme(0, key),
+        (Statistic::At(_), [row]) => at(*row, key),
         (Statistic::Rms, _) => {
             let squares: Vec<f64> = values.iter().map(|own| own * own).collect();
             let slope = |row: usize| 2.0 * values[row] * at(row, key);
@@ -196,7 +222,7 @@ fn figure_slopes(
         (Statistic::Mean, _) => mean_slope(values, |row| at(row, key), key, derived),
         (Statistic::Max | Statistic::Min | Statistic::MaxAbs | Statistic::Range | Statistic::At(_), _) => f64::NAN,
     };
-    (0..keys).map(one).collect()
+    (0..keys.len()).map(one).collect()
 }
 
 /// Derivative of the mean over time by the trapezoidal rule.

@@ -240,7 +240,7 @@ impl<const CHAINS: bool> WithSimd for Tiles<'_, '_, CHAINS> {
                 anchors.fill(cranks, groups, work);
             }
             let (tile, work) = (Tile::of(on, tile, cranks.len()), Tile::of(on, work, cranks.len()));
-            groups.move_links::<S, CHAINS>(asked.deepest, Reach, tile, work);
+            groups.move_links::<S, CHAINS, _>(asked.deepest, Reach, tile, work);
             if asked.deepest >= Stage::Reactions {
                 groups.load_joints::<S, CHAINS>(tile, work);
             }

@@ -1,6 +1,8 @@
 //! Compares the derivatives with difference quotients.
 //! For these quotients, the crate `precise` solves files with changed numbers.
 
+use std::f64::consts::TAU;
+
 use scenario::{CaseKey, KeySort, StartRequest};
 
 use super::*;
@@ -147,6 +149,24 @@ fn kinks_are_told() {
     let scenario = of_repository("crank_rocker");
     let found = sensitivity(&scenario, &question(&["maxabs:joint.O.fx_N - joint.O.fx_N"])).unwrap();
     assert!(found.figures[0].has_kink && found.figures[0].by[0].is_nan());
+    // The mass centre lies on the pivot at all instants. Away from it, its coordinate is a cosine, so that its maximum
+    // grows in both senses. The angular velocity is the same at all instants too, but so is its derivative.
+    let text = scenario.text.replace("mass_centre = { x_m = 0.0129978138701685", "mass_centre = { x_m = 0");
+    assert!(text != scenario.text);
+    let centred = Scenario::parse(&text, &scenario.path).unwrap();
+    let figures = ["max:link.crank.x_m", "range:link.crank.x_m", "max:link.crank.omega_rad_s"];
+    let keys = ["links.crank.mass_centre.x_m", "drive.speed_rpm"];
+    let asked = SensitivityQuestion { keys: keys.map(String::from).to_vec(), ..question(&figures) };
+    let found = sensitivity(&centred, &asked).unwrap();
+    let by = |index: usize| (found.figures[index].has_kink, found.figures[index].by.clone());
+    for index in [0, 1] {
+        assert!(matches!(by(index), (true, by) if by[0].is_nan() && by[1] == 0.0), "{:?}", found.figures[index]);
+    }
+    assert!(
+        matches!(by(2), (false, by) if by[0] == 0.0 && (by[1] - TAU / 60.0).abs() < 1e-12),
+        "{:?}",
+        found.figures[2]
+    );
     // The square of a sine has two equal maxima per turn.
     let found = sensitivity(&scenario, &question(&["max:sin(link.crank.angle_rad)^2", "max:point.A.y_m"])).unwrap();
     assert!(found.figures[0].rival.is_some(), "{:?}", found.figures[0]);

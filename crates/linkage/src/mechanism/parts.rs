@@ -26,8 +26,13 @@ impl Link {
     /// Largest distance between two points of the link (m).
     #[must_use]
     pub fn size(&self) -> f64 {
-        let pairs = self.points.iter().enumerate().flat_map(|(i, a)| self.points[i + 1..].iter().map(move |b| (a, b)));
-        pairs.map(|(a, b)| (a.local - b.local).norm_squared()).fold(0.0, f64::larger).sqrt()
+        let mut square = 0.0;
+        for (index, a) in self.points.iter().enumerate() {
+            for b in &self.points[index + 1..] {
+                square = (a.local - b.local).norm_squared().larger(square);
+            }
+        }
+        square.sqrt()
     }
 
     /// The lever arm of forces on the link (m): the largest distance between two points, mass centre included.

@@ -28,23 +28,27 @@ pub(super) fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> P
 impl Groups {
     /// Computes the motion of all links up to the stage `deepest`.
     /// Directions and rates of the driving links must already be in their columns.
-    /// The column [`Layout::reach`](super::poses::Layout::reach) becomes 0, or NaN for poses in which a group fails its
-    /// check.
+    /// Returns 0, or NaN if a group fails its check in any pose.
+    /// With [`DyadCheck::BY_POSE`], the column [`Layout::reach`](super::poses::Layout::reach) becomes 0, or NaN for
+    /// poses in which a group fails its check.
     ///
     /// Every step runs over all poses of the tile before the next step begins, so that the processor can work at
     /// several poses while it waits for a square root or a division.
     /// Cases with higher groups need `CHAINS`.
     #[inline(always)]
-    pub(super) fn move_links<S: Simd, const CHAINS: bool>(
+    pub(super) fn move_links<S: Simd, const CHAINS: bool, C: DyadCheck>(
         &self,
         deepest: Stage,
-        check: impl DyadCheck,
+        check: C,
         tile: Tile<S>,
         work: Tile<S>,
-    ) {
-        let reach = tile.columns.column(self.layout.reach());
-        for part in tile.parts() {
-            reach.put(0, part, Lanes::splat(reach.on, 0.0));
+    ) -> Lanes<S> {
+        let mut reach =
+            Reached { column: tile.columns.column(self.layout.reach()), all: Lanes::splat(tile.columns.on, 0.0) };
+        if C::BY_POSE {
+            for part in tile.parts() {
+                reach.column.put(0, part, reach.all);
+            }
         }
         for driver in &self.drivers {
             driver.turn(deepest, tile);
@@ -53,17 +57,18 @@ impl Groups {
             match group {
                 Part::Dyad(dyad) => {
                     let work = work.columns.adjacent::<OF_DYAD>(*first);
-                    dyad.move_links(deepest, check, tile, work, reach);
+                    dyad.move_links(deepest, check, tile, work, &mut reach);
                 }
                 Part::Chain(chain) if CHAINS => {
                     for part in tile.parts() {
                         let found = chain.turn(deepest, tile.window(part), work.window(part), *first);
-                        reach.put(0, part, reach.get(0, part) + found);
+                        reach.add::<C>(part, found);
                     }
                 }
                 Part::Chain(_) => unreachable!("{NO_CHAINS}"),
             }
         }
+        reach.all
     }
 
     /// Returns NaN for poses in which the angular velocity of a link with a moment of resistance may be a rounding
@@ -250,8 +255,28 @@ impl<S: Simd> DyadPose<S> {
 
 /// A check of every dyad in every pose.
 pub(super) trait DyadCheck: Copy {
+    /// Whether the result for every pose is wanted, and not only whether all poses pass.
+    const BY_POSE: bool;
+
     /// 0, or NaN for poses that fail the check. `omega` are the angular velocities of the dyad's links (rad/s).
     fn of<S: Simd>(self, dyad: &Dyad, pose: &DyadPose<S>, omega: [Lanes<S>; 2]) -> Lanes<S>;
+}
+
+/// The results of the checks in a tile.
+struct Reached<'a, S: Simd> {
+    column: Columns<'a, S>,
+    /// 0, or NaN if a check has failed.
+    all: Lanes<S>,
+}
+
+impl<S: Simd> Reached<'_, S> {
+    #[inline(always)]
+    fn add<C: DyadCheck>(&mut self, part: usize, found: Lanes<S>) {
+        self.all = self.all + found;
+        if C::BY_POSE {
+            self.column.put(0, part, self.column.get(0, part) + found);
+        }
+    }
 }
 
 /// Only whether the dyad can be assembled, and is not singular.
@@ -259,6 +284,8 @@ pub(super) trait DyadCheck: Copy {
 pub(super) struct Reach;
 
 impl DyadCheck for Reach {
+    const BY_POSE: bool = true;
+
     #[inline(always)]
     fn of<S: Simd>(self, dyad: &Dyad, pose: &DyadPose<S>, [w1, _]: [Lanes<S>; 2]) -> Lanes<S> {
         let (regular, singular) = (Lanes::splat(w1.on, 0.0), Lanes::splat(w1.on, f64::NAN));
@@ -280,6 +307,8 @@ pub(super) struct Clearance {
 }
 
 impl DyadCheck for Clearance {
+    const BY_POSE: bool = false;
+
     /// 0 where the dyad is clear, elsewhere NaN.
     #[inline(always)]
     fn of<S: Simd>(self, dyad: &Dyad, pose: &DyadPose<S>, [w1, w2]: [Lanes<S>; 2]) -> Lanes<S> {
@@ -301,7 +330,7 @@ impl Dyad {
         check: impl DyadCheck,
         tile: Tile<S>,
         work: Columns<S>,
-        reach: Columns<S>,
+        reach: &mut Reached<S>,
     ) {
         let [first, second] = &self.arms;
         // The equations are compiled for every combination, so that a joint at rest costs nothing.
@@ -345,14 +374,14 @@ impl Dyad {
     /// Computes the motion of both links from the positions of the joints. The origins of the links are at the outer
     /// joints. The operations and their order are the same as in [`crate::assur::groups::Rrr`].
     #[inline(always)]
-    fn turn<S: Simd>(
+    fn turn<S: Simd, C: DyadCheck>(
         &self,
         deepest: Stage,
-        check: impl DyadCheck,
+        check: C,
         tile: Tile<S>,
         outer: (impl OuterJoint<S>, impl OuterJoint<S>),
         work: Columns<S>,
-        reach: Columns<S>,
+        reach: &mut Reached<S>,
     ) {
         let [first, second] = &self.arms;
         let (link1, link2) = (tile.columns.link(first.body.link), tile.columns.link(second.body.link));
@@ -373,7 +402,7 @@ impl Dyad {
             }
             link1.put(deepest, part, &first.motion(r1, base1, [omega[0], alpha[0]]));
             link2.put(deepest, part, &second.motion(r2, base2, [omega[1], alpha[1]]));
-            reach.put(0, part, reach.get(0, part) + check.of(self, &pose, omega));
+            reach.add::<C>(part, check.of(self, &pose, omega));
         }
     }
 

@@ -38,9 +38,13 @@ impl Body {
     /// Computes the resultant of all known forces on the link and their moment about the point `local` of the link.
     #[inline(always)]
     pub(super) fn load_about<S: Simd>(&self, local: Vec2, gravity: Vec2, tile: Tile<S>, sum: LoadColumns<S>) {
-        let (link, pole) = (tile.columns.link(self.link), sum.0.adjacent::<2>(3));
-        for part in tile.parts() {
-            pole.put_vector(0, part, link.get(part).point(local));
+        let (link, mut pole) = (tile.columns.link(self.link), sum.0.adjacent::<2>(3));
+        if local == Vec2::zeros() {
+            pole = link.origin();
+        } else {
+            for part in tile.parts() {
+                pole.put_vector(0, part, link.get(part).point(local));
+            }
         }
         self.load(gravity, tile, pole, sum);
     }

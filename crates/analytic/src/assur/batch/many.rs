@@ -10,7 +10,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::STEP;
 use super::equations::Clearance;
 use super::groups::Groups;
-use super::lanes::{AlignedNumbers, Lanes, TILE, Tile, TileColumn};
+use super::lanes::{AlignedNumbers, Columns, Lanes, TILE, Tile, TileColumn};
 use super::poses::{DIRECTION, Layout};
 use super::tally::PoseTally;
 use crate::assur::groups::SolutionPlan;
@@ -166,7 +166,7 @@ impl CaseBatch {
     /// Returns NaN where a dead point may be near, or the direction of a resistance is uncertain; 0 elsewhere.
     #[inline(always)]
     fn solve_tile<S: Simd>(&mut self, on: S, deepest: Stage, crank: Option<usize>) -> Lanes<S> {
-        let CaseBatch { groups, cranks, start, pace, tile, work, layout, .. } = self;
+        let CaseBatch { groups, cranks, start, pace, tile, work, .. } = self;
         let crank = crank.map_or(&*start, |index| &cranks[index]);
         let direction = (groups.drivers[0].body.link + DIRECTION) * TILE;
         for (column, values) in tile[direction..].chunks_exact_mut(TILE).zip(&crank.direction) {
@@ -174,14 +174,9 @@ impl CaseBatch {
         }
         let (tile, work) = (Tile::of(on, tile, crank.rows), Tile::of(on, work, crank.rows));
         let check = Clearance { pace: *pace, least: CLEAR_SINE, share: CLEAR_CHANGE };
-        groups.move_links::<S, false>(deepest, check, tile, work);
+        let mut doubt = groups.move_links::<S, false, _>(deepest, check, tile, work);
         if deepest >= Stage::Reactions {
             groups.load_joints::<S, false>(tile, work);
-        }
-        let reach = tile.columns.column(layout.reach());
-        let mut doubt = Lanes::splat(on, 0.0);
-        for part in tile.parts() {
-            doubt = doubt + reach.get(0, part);
         }
         if deepest >= Stage::Reactions && groups.is_resisted {
             for part in tile.parts() {
@@ -200,7 +195,8 @@ impl WithSimd for AllTiles<'_> {
         let AllTiles { batch, deepest, tallies } = self;
         if tallies.iter().any(PoseTally::needs_start) {
             batch.solve_tile(on, Stage::Positions, None);
-            if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(&batch.tile))) {
+            let tile = Columns::of(on, &mut batch.tile);
+            if !(batch.is_ascending && tallies.iter_mut().all(|own| own.begin(tile))) {
                 return false;
             }
         }
@@ -209,10 +205,12 @@ impl WithSimd for AllTiles<'_> {
         let mut doubt = Lanes::splat(on, 0.0);
         for index in 0..batch.cranks.len() {
             doubt = doubt + batch.solve_tile(on, deepest, Some(index));
-            let crank = &batch.cranks[index];
+            let CaseBatch { cranks, tile, values, .. } = &mut *batch;
+            let crank = &cranks[index];
             let rows = index * TILE..index * TILE + crank.rows;
+            let (tile, values) = (Tile::of(on, tile, crank.rows), Columns::of(on, &mut values.0));
             for own in &mut *tallies {
-                own.add(on, rows.clone(), &crank.angles, &mut batch.tile, &mut batch.values);
+                own.add(rows.clone(), &crank.angles, tile, values);
             }
         }
         (0..S::F64_LANES).all(|lane| doubt.number(lane) == 0.0) && tallies.iter().all(PoseTally::is_finite)

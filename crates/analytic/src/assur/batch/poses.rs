@@ -248,7 +248,19 @@ impl<S: Simd> LinkMotion<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkColumns<'a, S: Simd>(Columns<'a, S>);
 
-impl<S: Simd> LinkColumns<'_, S> {
+impl<'a, S: Simd> LinkColumns<'a, S> {
+    /// The link's direction in one row.
+    pub(super) fn direction(self, row: usize) -> Vec2 {
+        let v = self.0.vector(DIRECTION, row / S::F64_LANES);
+        Vec2::new(v.x.number(row % S::F64_LANES), v.y.number(row % S::F64_LANES))
+    }
+
+    /// The columns of the link's origin.
+    #[inline(always)]
+    pub(super) fn origin(self) -> Columns<'a, S> {
+        self.0.adjacent::<2>(ORIGIN)
+    }
+
     #[inline(always)]
     pub(super) fn get(self, part: usize) -> LinkMotion<S> {
         LinkMotion {

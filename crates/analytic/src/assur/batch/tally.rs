@@ -4,7 +4,7 @@ use std::array;
 use std::ops::Range;
 
 use super::lanes::{Columns, Lanes, TILE, Tile, TileColumn};
-use super::poses::{ALPHA, DIRECTION, Layout, OMEGA};
+use super::poses::{ALPHA, Layout, LinkColumns, OMEGA};
 use crate::assur::turns::{crossing, principal};
 use linkage::case::Case;
 use linkage::math::tally::{LANES, LanePeak, Tally};
@@ -161,38 +161,28 @@ impl PoseTally {
 
     /// Reads the start pose. Returns `false` if the link's direction in this pose is nearly -x, because the number of
     /// whole turns is then uncertain.
-    pub(super) fn begin(&mut self, tile: &[f64]) -> bool {
+    pub(super) fn begin<S: Simd>(&mut self, tile: Columns<S>) -> bool {
         let Reading::Angle(first, last, _) = &mut self.reading else { return true };
-        *last = direction(tile, *first, 0);
+        *last = tile.link(*first).direction(0);
         last.x > 0.0 || last.y.abs() > 1e-6
     }
 
     /// Adds the rows of a tile. The values have the same bits as those of the [sampler](linkage::solver::Sampler).
-    /// `angles` are the angles of the crank, `tile` has the columns of the tile, and `values` is working memory.
+    /// `angles` are the angles of the crank, and `values` is one column of working memory.
     #[inline(always)]
-    pub(super) fn add<S: Simd>(
-        &mut self,
-        on: S,
-        rows: Range<usize>,
-        angles: &TileColumn,
-        tile: &mut [f64],
-        values: &mut TileColumn,
-    ) {
-        if let Reading::Angle(first, last, turns) = &mut self.reading {
-            with_turns(*first, last, turns, tile, &mut values.0[..rows.len()]);
-            // Unused rows repeat the last value.
-            let (last, unused) = (values.0[rows.len() - 1], rows.len()..rows.len().next_multiple_of(LANES));
-            values.0[unused].fill(last);
-        } else if let Reading::Given = self.reading {
-            *values = *angles;
-        }
-        let (tile, values) = (Tile::of(on, tile, rows.len()), Columns::of(on, &mut values.0));
-        let (unit, blocks) = (self.unit, rows.len().div_ceil(LANES).min(TILE / LANES));
+    pub(super) fn add<S: Simd>(&mut self, rows: Range<usize>, angles: &TileColumn, tile: Tile<S>, values: Columns<S>) {
+        let (unit, blocks, on) = (self.unit, rows.len().div_ceil(LANES).min(TILE / LANES), values.on);
         // Writes the values of all rows. A closure would not be vectorised.
         macro_rules! each {
             (|$part:ident| $value:expr) => {
-                for $part in tile.parts() {
-                    values.put(0, $part, $value);
+                if unit == 1.0 {
+                    for $part in tile.parts() {
+                        values.put(0, $part, $value);
+                    }
+                } else {
+                    for $part in tile.parts() {
+                        values.put(0, $part, $value / unit);
+                    }
                 }
             };
         }
@@ -244,12 +234,13 @@ impl PoseTally {
                     a.cross(b).abs() / lengths
                 });
             }
-            Reading::Given | Reading::Angle(..) => {}
+            Reading::Given => each!(|part| Lanes::of(on, &angles.0, part)),
+            Reading::Angle(first, ref mut last, ref mut turns) => {
+                let angles = with_turns(tile.columns.link(first), rows.len(), last, turns);
+                each!(|part| Lanes::of(on, &angles.0, part));
+            }
         }
-        if unit != 1.0 {
-            each!(|part| values.get(0, part) / unit);
-        }
-        self.count(on, rows, blocks, OneColumn(values.column(0)));
+        self.count(on, rows, blocks, OneColumn(values));
     }
 
     /// [`Tally::add`] for the rows of a tile. They fill `blocks` blocks of eight poses.
@@ -435,18 +426,15 @@ fn raise<S: Simd, Of: Score>(
     sums.put(fault);
 }
 
-/// Direction of a link in a row of a tile.
-fn direction(tile: &[f64], first: usize, row: usize) -> Vec2 {
-    let at = |column: usize| tile[(first + column) * TILE + row];
-    Vec2::new(at(DIRECTION), at(DIRECTION + 1))
-}
-
-/// Angles of a link in a tile, as [`Turns`](crate::assur::turns::Turns) counts them.
-fn with_turns(first: usize, last: &mut Vec2, turns: &mut f64, tile: &[f64], angles: &mut [f64]) {
+/// Angles of a link in the first `rows` rows of a tile, as [`Turns`](crate::assur::turns::Turns) counts them.
+/// Further rows repeat the last angle.
+fn with_turns<S: Simd>(link: LinkColumns<S>, rows: usize, last: &mut Vec2, turns: &mut f64) -> TileColumn {
+    let mut angles = [0.0; TILE];
     for (row, angle) in angles.iter_mut().enumerate() {
-        let now = direction(tile, first, row);
+        let now = if row < rows { link.direction(row) } else { *last };
         *turns += crossing(*last, now);
         *last = now;
         *angle = principal(now) + std::f64::consts::TAU * *turns;
     }
+    TileColumn(angles)
 }
