@@ -11,6 +11,7 @@ use super::output;
 use super::outputs::{Outputs, results};
 use super::progress::Bar;
 use crate::draw::{Drawn, Medium, PictureOptions, picture};
+use crate::plain::cells::counted;
 use crate::report::sweep as report;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::cores;
@@ -140,7 +141,7 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
     let mut summary = None;
     if !store.is_complete() {
         let cases = args.shard.unwrap_or(Shard::WHOLE).cases(&plan);
-        let mut bar = Bar::new(&sentences::cases_of(&cases));
+        let mut bar = Bar::new(&counted(cases as usize, "case"));
         let (tally, found) = run(&plan, &store, args.shard, args.jobs.unwrap_or(cores()), goal, &mut |tally| {
             bar.at(tally.cases() as f64 / cases as f64);
             ControlFlow::Continue(())
@@ -156,13 +157,7 @@ pub(super) fn sweep(args: &Args) -> Result<u8> {
         }
     }
     let summary = summary.map_or_else(|| SweepSummary::of(&plan, &store.table(), goal), Ok)?;
-    let code = told(&plan, &summary, goal, &store)?;
-    if args.outputs.of(Sweeps::Html).next().is_some() {
-        let (title, drawings) = drawn(&plan, &summary)?;
-        let page = report::page(&plan, &summary, goal, &title, &drawings);
-        args.outputs.of(Sweeps::Html).try_for_each(|to| output::write(&page, to))?;
-    }
-    Ok(code)
+    told(&plan, &summary, goal, &store, args.outputs.of(Sweeps::Html))
 }
 
 /// The exit code of a sweep. Names the case whose proof disagrees, if there is one.
@@ -188,26 +183,40 @@ fn file(plan: &SweepPlan) -> String {
 
 /// The `--set` options that give another command the numbers of a case.
 fn sets(plan: &SweepPlan, values: &[f64]) -> String {
-    let set = plan.set.iter().cloned().chain(plan.setting(values));
+    let set = plan.set.iter().cloned().chain(plan.design.setting(values));
     set.map(|(key, value)| format!(" --set {key}={value:?}")).collect()
 }
 
-/// Prints the summary of a sweep. Returns the exit code.
-pub(super) fn told(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, store: &SweepStore) -> Result<u8> {
+/// Prints the summary of a sweep, and writes its page to the files `pages`. Returns the exit code.
+pub(super) fn told<'p>(
+    plan: &SweepPlan,
+    summary: &SweepSummary,
+    goal: Goal,
+    store: &SweepStore,
+    pages: impl Iterator<Item = &'p Path>,
+) -> Result<u8> {
     let next = summary.best.first().map(|row| sentences::repeat_a_case(&file(plan), &sets(plan, &row.values)));
     output::print(&report::text(plan, summary, goal, &store.table(), &next.unwrap_or_default(), output::width()))?;
-    verdict(plan, summary.disagreement)
+    let code = verdict(plan, summary.disagreement)?;
+    let mut pages = pages.peekable();
+    if pages.peek().is_some() {
+        let (title, drawings) = drawn(plan, summary)?;
+        let page = report::page(plan, summary, goal, &title, &drawings);
+        pages.try_for_each(|to| output::write(&page, to))?;
+    }
+    Ok(code)
 }
 
 /// Title of the scenario, and the drawings of the best cases.
 fn drawn(plan: &SweepPlan, summary: &SweepSummary) -> Result<(String, Vec<String>)> {
     let family = plan.family()?;
-    let mut drawings = Vec::new();
+    let (mut title, mut drawings) = (None, Vec::new());
     for row in &summary.best {
-        let own = family.member(&plan.setting(&row.values))?;
+        let own = family.member(&plan.design.setting(&row.values))?;
+        title = Some(own.title.clone());
         let wish = PictureOptions::default();
         let drawn = Drawn::of(Scenario { title: String::new(), ..own }, &wish, Medium::Svg)?;
         drawings.push(String::from_utf8_lossy(&picture(&[drawn], &wish, Medium::Svg)?).into_owned());
     }
-    Ok((family.member(&[])?.title, drawings))
+    Ok((title.map_or_else(|| family.member(&[]).map(|own| own.title), Ok)?, drawings))
 }

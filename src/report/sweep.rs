@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::html::{escaped, filled};
-use crate::plain::cells::{fitted, trimmed};
+use crate::plain::cells::{counted, fitted, trimmed};
 use prover::numbers::{significant, with_unit};
 use sweep::{FigureSpread, Goal, Shard, SweepPlan, SweepRow, SweepSummary, SweepTally};
 
@@ -25,9 +25,9 @@ pub(crate) fn of_shard(tally: &SweepTally, shard: Shard, directory: &Path) -> St
         &shard.number,
         &shard.count,
         &directory.display(),
-        &done,
+        &counted(done as usize, "new case"),
         &tally.refused,
-        &tally.stored,
+        &counted(tally.stored as usize, "case"),
     ) + "\n"
 }
 
@@ -37,9 +37,9 @@ fn cells(spread: Option<FigureSpread>) -> [String; 4] {
 }
 
 /// The heading of the best cases.
-fn heading(plan: &SweepPlan, summary: &SweepSummary, goal: Goal) -> String {
+fn heading(plan: &SweepPlan, goal: Goal) -> String {
     let end = if goal.is_largest { sentences::LARGEST } else { sentences::SMALLEST };
-    sentences::best_cases(&summary.best.len(), &end, &plan.figures[goal.figure].text)
+    sentences::best_cases(&end, &plan.figures[goal.figure].text)
 }
 
 /// The summary for people. `next` is the command that proves the best case.
@@ -51,7 +51,8 @@ pub(crate) fn text(
     next: &str,
     width: Option<usize>,
 ) -> String {
-    let mut out = sentences::cases_are_in(&table.display(), &summary.cases, &(summary.cases - summary.refused)) + "\n";
+    let (cases, solved) = (counted(summary.cases as usize, "case"), summary.cases - summary.refused);
+    let mut out = sentences::cases_are_in(&table.display(), &cases, &solved) + "\n";
     if summary.refused > 0 {
         out += &(sentences::cases_refused(&summary.refused) + "\n");
         let mut reasons: Vec<&(String, u64)> = summary.reasons.values().collect();
@@ -60,11 +61,15 @@ pub(crate) fn text(
             let _ = writeln!(out, "  {count}  {reason}");
         }
         if reasons.len() > REASONS {
-            let _ = writeln!(out, "  {}", sentences::and_further_reasons(&(reasons.len() - REASONS)));
+            let _ = writeln!(
+                out,
+                "  {}",
+                sentences::and_further_reasons(&counted(reasons.len() - REASONS, "further reason"))
+            );
         }
     }
     for (verdict, count) in &summary.verdicts {
-        out += &(sentences::proofs_end_in(count, verdict) + "\n");
+        out += &(sentences::proofs_end_in(&counted(*count as usize, "proof"), verdict) + "\n");
     }
     let mut spreads = fitted("figure|unit|smallest>|largest>|mean>|standard deviation>", width);
     for ((figure, unit), spread) in plan.figures.iter().zip(&plan.units).zip(&summary.figures) {
@@ -73,7 +78,7 @@ pub(crate) fn text(
     let _ = write!(out, "\n{}", trimmed(&spreads));
     if !summary.best.is_empty() {
         let figure = &plan.figures[goal.figure].text;
-        let _ = write!(out, "\n\n{}\n", heading(plan, summary, goal));
+        let _ = write!(out, "\n\n{}\n", heading(plan, goal));
         let axes = plan.design.axes().iter().map(|axis| format!("|{}>", axis.key));
         let mut best = fitted(&format!("case>{}|{figure}>", axes.collect::<String>()), width);
         for row in &summary.best {
@@ -111,7 +116,7 @@ pub(crate) fn page(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, title: 
         format!("<tr><th>{}</th><td>{}</td>{cells}</tr>", escaped(&figure.text), escaped(unit))
     });
     let solved = summary.cases - summary.refused;
-    let mut count = sentences::cases_of_which_solved(&summary.cases, &solved);
+    let mut count = sentences::cases_of_which_solved(&counted(summary.cases as usize, "case"), &solved);
     let lines = lines(summary);
     if lines.len() as u64 != solved {
         count += &sentences::the_lines_show(&lines.len());
@@ -122,7 +127,7 @@ pub(crate) fn page(plan: &SweepPlan, summary: &SweepSummary, goal: Goal, title: 
         ("axes", escaped(&plan.design.axes().iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))),
         ("lines", parallel(plan, &lines, goal)),
         ("spread", spread.collect()),
-        ("heading", escaped(&heading(plan, summary, goal))),
+        ("heading", escaped(&heading(plan, goal))),
         ("best", best),
     ];
     filled(include_str!("sweep/page.html"), &slots.each_ref().map(|(name, text)| (*name, text.as_str())))

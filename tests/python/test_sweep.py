@@ -123,14 +123,18 @@ def test_a_temporary_directory_goes_with_the_object(four_bar):
     assert not os.path.exists(directory) and stream.num_rows == 3
 
 
-def test_proofs_are_taken_and_stop_the_sweep_if_they_disagree(four_bar):
+def test_proofs_are_taken_and_stop_the_sweep_if_they_disagree(four_bar, tmp_path):
     given = {"vary": {"crank_mm": "30:40:4"}, "figures": "maxabs:drive.torque_N_m", "prove_every": 2}
     done = four_bar.sweep(**given)
     assert done.verdicts() == {"agree": 2} and done.table()["proof"] == ["agree", None, "agree", None]
     wrong = linkproof.Scenario.from_text(four_bar.text.replace("2*atan2(q + sqrt", "2*atan2(q - sqrt"))
     with pytest.raises(linkproof.NumericError, match="case 0 disagrees") as caught:
-        wrong.sweep(**given, jobs=1)
+        wrong.sweep(**given, jobs=1, out=tmp_path)
     assert 'scenario.set({"crank_mm": 30.0}).prove()' in caught.value.help and caught.value.key == "prove_every"
+    # The joined table tells the case again.
+    assert linkproof.merge(tmp_path).verdicts() == {"disagree": 2}
+    with pytest.raises(linkproof.NumericError, match="case 0 disagrees"):
+        wrong.sweep(**given, out=tmp_path)
 
 
 def refused(call, *parts, key=None, kind=linkproof.InputError):

@@ -145,6 +145,21 @@ fn impossible_cases_are_refused_with_their_reasons() {
     assert!(text(&rows[1], "reason").contains("cannot be assembled"), "{rows:?}");
 }
 
+#[test]
+fn regress_numbers_of_the_file_that_no_case_has_need_not_assemble() {
+    let place = Place::empty();
+    place.ok(FOUR_BAR);
+    let text = fs::read_to_string(place.path("four_bar.toml")).unwrap();
+    fs::write(place.path("long.toml"), text.replace("crank_mm = 40", "crank_mm = 400")).unwrap();
+    let figure = "--figure max:joint.A.f_N";
+    let sweep = |name: &str| {
+        place.ok(&format!("sweep {name}.toml --vary crank_mm=20:40:5 {figure} -o {name} -o {name}.html"));
+        figures(&place.path(&format!("{name}/cases.parquet")), "max:joint.A.f_N")
+    };
+    assert_eq!(sweep("long"), sweep("four_bar"));
+    place.refused(&format!("sweep long.toml --vary coupler_mm=20:40:5 {figure} -o none"), &["cannot be assembled"]);
+}
+
 /// Transmission angle and range of motion, compared with closed forms of the four-bar (Freudenstein).
 #[test]
 fn figures_of_the_whole_mechanism_are_those_of_its_geometry() {

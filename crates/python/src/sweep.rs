@@ -33,9 +33,7 @@ impl SweepWish {
         let shard = self.shard.unwrap_or(Shard::WHOLE);
         let cases = shard.cases(&plan);
         let mut tally = SweepTally::default();
-        if store.is_complete() {
-            tally.stored = cases;
-        } else if !self.plan_only {
+        if !self.plan_only || store.is_complete() {
             let mut progress = |tally: &SweepTally| tell((tally.cases(), cases));
             (tally, _) = run(&plan, &store, self.shard, self.jobs, Goal::default(), &mut progress)?;
             if let Some(case) = tally.disagreement {

@@ -120,6 +120,20 @@ impl SweepDesign {
         self.kind
     }
 
+    /// The varied keys with their values.
+    #[must_use]
+    pub fn setting(&self, values: &[f64]) -> Vec<(String, f64)> {
+        self.axes.iter().zip(values).map(|(axis, value)| (axis.key.clone(), *value)).collect()
+    }
+
+    /// The varied keys with their values in case `index`.
+    #[must_use]
+    pub fn setting_of(&self, index: u64) -> Vec<(String, f64)> {
+        let mut values = vec![0.0; self.axes.len()];
+        self.values(index, &mut values);
+        self.setting(&values)
+    }
+
     /// Writes the values of case `index` into `values`, one for each axis, in the units of the keys.
     pub fn values(&self, index: u64, values: &mut [f64]) {
         let axes = self.axes.iter().enumerate();

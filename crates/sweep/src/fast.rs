@@ -12,7 +12,8 @@ use linkage::math::KeepNan;
 use linkage::math::tally::{LanePeak, Tally};
 use linkage::trajectory::{OfDrive, OfJoint, OfLink, Reading, Stage};
 use scenario::{
-    CaseFigure, Claim, FigureGrid, FigureKind, PrintedChannel, Renumbering, ScenarioFamily, Statistic, TurnFigure,
+    CaseFigure, Claim, FigureGrid, FigureKind, PrintedChannel, Renumbering, Scenario, ScenarioFamily, Statistic,
+    TurnFigure,
 };
 
 use crate::axis::SweepAxis;
@@ -51,11 +52,16 @@ struct Figures<'a> {
 }
 
 impl FastCases {
-    /// Prepares the cases of a sweep. `None` if the cases cannot be solved in batches.
-    pub(crate) fn of(axes: &[SweepAxis], figures: &[CaseFigure], family: &ScenarioFamily) -> Option<FastCases> {
-        let member = family.member(&[]).ok()?;
+    /// Prepares the cases of a sweep; `member` is a scenario of the family. `None` if the cases cannot be solved in
+    /// batches.
+    pub(crate) fn of(
+        axes: &[SweepAxis],
+        figures: &[CaseFigure],
+        family: &ScenarioFamily,
+        member: &Scenario,
+    ) -> Option<FastCases> {
         let keys: Vec<String> = axes.iter().map(|axis| axis.key.clone()).collect();
-        let renumbering = Renumbering::of(family, &keys, &member)?;
+        let renumbering = Renumbering::of(family, &keys, member)?;
         let case = &member.case;
         let grid = FigureGrid::of(&case.grid.times, case.crank().input, &case.grid.inputs);
         let mut reading = Figures { case, grid, tallies: Vec::new(), deepest: Stage::Positions };

@@ -77,8 +77,10 @@ impl SweepPlan {
         prove_every: Option<u64>,
         part: Option<u64>,
     ) -> Result<SweepPlan> {
-        let asked = StartRequest { set: set.clone(), ..StartRequest::default() };
-        let scenario = Scenario::parse_as(&text, path, &asked)?;
+        let scenario = assembled(&design, |values| {
+            let set = set.iter().cloned().chain(values).collect();
+            Scenario::parse_as(&text, path, &StartRequest { set, ..StartRequest::default() })
+        })?;
         if figures.is_empty() {
             return Err(Error::new(ErrorKind::Input, sentences::NO_FIGURE_IS_WANTED).help(CaseFigure::HELP));
         }
@@ -184,18 +186,10 @@ impl SweepPlan {
         axes.chain(figures.zip(self.units.iter().map(String::as_str)))
     }
 
-    /// The varied keys with the values of a case.
-    #[must_use]
-    pub fn setting(&self, values: &[f64]) -> Vec<(String, f64)> {
-        self.design.axes().iter().zip(values).map(|(axis, value)| (axis.key.clone(), *value)).collect()
-    }
-
     /// The keys and values of case `index`, including those that are the same in all cases.
     #[must_use]
     pub fn setting_of(&self, index: u64) -> Vec<(String, f64)> {
-        let mut values = vec![0.0; self.design.axes().len()];
-        self.design.values(index, &mut values);
-        self.set.iter().cloned().chain(self.setting(&values)).collect()
+        self.set.iter().cloned().chain(self.design.setting_of(index)).collect()
     }
 
     /// A solver for the cases of this plan.
@@ -204,7 +198,8 @@ impl SweepPlan {
     /// The errors of [`SweepPlan::family`].
     pub fn solver(&self) -> Result<CaseSolver<'_>> {
         let family = self.family()?;
-        let fast = FastCases::of(self.design.axes(), &self.figures, &family);
+        let member = assembled(&self.design, |values| family.member(&values)).ok();
+        let fast = member.and_then(|member| FastCases::of(self.design.axes(), &self.figures, &family, &member));
         Ok(CaseSolver { plan: self, family, fast })
     }
 }
@@ -240,7 +235,7 @@ impl CaseSolver<'_> {
             return CaseResult { refusal: None, verdict: None };
         }
         figures.fill(f64::NAN);
-        let scenario = match self.family.member(&plan.setting(values)) {
+        let scenario = match self.family.member(&plan.design.setting(values)) {
             Ok(scenario) => scenario,
             Err(error) => return CaseResult { refusal: Some(one_line(error.message())), verdict: None },
         };
@@ -261,6 +256,22 @@ impl CaseSolver<'_> {
 /// the list of row groups at the end of the table. A part fits into memory, and a stop loses only a part per thread.
 fn usual_part(cases: u64) -> u64 {
     (cases / 64).clamp(64, (cases / 10_000).clamp(20_000, 1_000_000))
+}
+
+/// Largest number of cases that are tried if the numbers of the file cannot be assembled.
+const TRIED: u64 = 1000;
+
+/// A scenario of a sweep. The scenario has the numbers of the file. If these cannot be assembled, it has the numbers of
+/// the first case that can.
+fn assembled(design: &SweepDesign, scenario: impl Fn(Vec<(String, f64)>) -> Result<Scenario>) -> Result<Scenario> {
+    let of_file = scenario(Vec::new());
+    match of_file {
+        Err(error) if error.kind() == ErrorKind::Geometry => {
+            let mut cases = (0..design.cases().min(TRIED)).map(|case| scenario(design.setting_of(case)));
+            cases.find_map(Result::ok).ok_or(error)
+        }
+        of_file => of_file,
+    }
 }
 
 /// A message on one line.

@@ -76,7 +76,7 @@ impl SweepTally {
 /// After every part, `progress` is called with the numbers of finished cases.
 /// If `progress` returns `Break`, the sweep stops.
 /// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
-/// If the proof of a stored case disagrees, no further case is solved.
+/// If the proof of a stored case disagrees, no further case is solved. If the table is joined already, no case is solved.
 /// Without `shard`, the parts are joined to one table while further parts are solved.
 /// The summary is that of [`SweepSummary::of`] with the goal `goal`. It is `None` unless this call has solved all cases
 /// and joined them.
@@ -91,6 +91,13 @@ pub fn run(
     goal: Goal,
     progress: &mut dyn FnMut(&SweepTally) -> ControlFlow<()>,
 ) -> Result<(SweepTally, Option<SweepSummary>)> {
+    if store.is_complete() {
+        let is_proven = plan.prove_every.is_some();
+        let summary = is_proven.then(|| SweepSummary::of(plan, &store.table(), goal)).transpose()?;
+        let disagreement = summary.and_then(|own| own.disagreement);
+        let stored = shard.unwrap_or(Shard::WHOLE).cases(plan);
+        return Ok((SweepTally { stored, disagreement, ..SweepTally::default() }, None));
+    }
     let (stored, open): (Vec<u64>, Vec<u64>) =
         shard.unwrap_or(Shard::WHOLE).parts(plan).partition(|part| store.has(*part));
     let mut tally = SweepTally { stored: cases_of(plan, stored.iter().copied()), ..SweepTally::default() };
