@@ -18,6 +18,7 @@ mod tolerance;
 use crate::sentences;
 use std::collections::BTreeMap;
 
+use formula::NodeShape;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -58,8 +59,18 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
     for (figure, claim) in question.figures.iter().zip(&claims) {
         let values = scenario::sampled_values(claim, &run)?;
         let found = figure.of(&run, &values)?;
-        let tied = found.rows.iter().map(|row| plateau(*row, &values, &run)).collect();
-        sampled.push(Sampled { found, tied, values });
+        let around = match figure.statistic {
+            Statistic::At(_) => found.rows.iter().map(|row| vec![*row]).collect(),
+            Statistic::Max
+            | Statistic::Min
+            | Statistic::MaxAbs
+            | Statistic::Range
+            | Statistic::Mean
+            | Statistic::Rms => found.rows.iter().map(|row| plateau(*row, &values, &run, ROUNDING)).collect(),
+        };
+        let is_magnitude = matches!(&claim.channels[..], [(_, own)] if own.magnitude)
+            && matches!(claim.tree.shape, NodeShape::Name(_));
+        sampled.push(Sampled { found, around, values, is_magnitude });
     }
     let rows = rows(&sampled, case.grid.len());
     let derived = derived(case, slopes, &chosen, &claims, &rows, by_input)?;
@@ -139,9 +150,11 @@ fn claim(figure: &TurnFigure, case: &Case) -> Result<Claim> {
 /// A figure with the values of its quantity in all rows.
 struct Sampled {
     found: SampledFigure,
-    /// For each row of `found`: the successive instants with the same value.
-    tied: Vec<Vec<usize>>,
+    /// For each row of `found`: the successive instants with nearly the same value.
+    around: Vec<Vec<usize>>,
     values: Vec<f64>,
+    /// Whether the quantity is the magnitude of a vector.
+    is_magnitude: bool,
 }
 
 /// The rows that determine the figures, in ascending order. If any figure is a mean or a root mean square, every row
@@ -150,7 +163,7 @@ fn rows(sampled: &[Sampled], count: usize) -> Vec<usize> {
     if sampled.iter().any(|own| own.found.rows.is_empty()) {
         return (0..count).collect();
     }
-    let mut rows: Vec<usize> = sampled.iter().flat_map(|own| own.tied.iter().flatten().copied()).collect();
+    let mut rows: Vec<usize> = sampled.iter().flat_map(|own| own.around.iter().flatten().copied()).collect();
     rows.sort_unstable();
     rows.dedup();
     rows
@@ -162,6 +175,13 @@ const AGREEMENT: f64 = 1e-6;
 /// Largest difference that counts as rounding, in the unit of the figure. Quantities that are zero in exact arithmetic
 /// have such values.
 const ROUNDING: f64 = 1e-9;
+
+/// Largest magnitude of a vector that counts as zero, divided by the largest magnitude.
+const ZERO: f64 = 1e-12;
+
+/// Change of a key, divided by its value, that counts as small. A change that is a thousand times smaller than any
+/// tolerance must not shift an extreme.
+const SMALL_CHANGE: f64 = 1e-9;
 
 /// Checks that the solution in dual numbers has the values of side 1.
 /// If the values differed, the derivatives would belong to another mechanism.
@@ -192,27 +212,33 @@ fn figure_slopes(
     derived: &Derived,
     keys: &[CaseKey],
 ) -> Vec<f64> {
-    let Sampled { found, tied, values } = sampled;
+    let Sampled { found, around, values, is_magnitude } = sampled;
+    let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
     let at = |row: usize, key: usize| derived.at(index, row).slopes[key];
-    // The effect of a change of a key by its value; by one unit if the value is zero.
-    let weight = |key: usize| if keys[key].value == 0.0 { 1.0 } else { keys[key].value.abs() };
-    let largest = |rows: &[usize], of: &dyn Fn(usize) -> f64| {
-        rows.iter().fold(0.0, |most: f64, row| most.larger_number(of(*row).abs()))
-    };
-    let effect = (0..keys.len()).map(|key| weight(key) * largest(&tied.concat(), &|row| at(row, key)));
-    let effect = effect.fold(found.value.abs(), f64::larger);
-    // The derivative at the extreme number `place`; NaN if the derivatives at equal successive instants differ.
+    let is_kink = |row: usize| *is_magnitude && values[row] <= ZERO * scale;
+    // The size of a key; one unit if its value is zero.
+    let size = |key: usize| if keys[key].value == 0.0 { 1.0 } else { keys[key].value.abs() };
+    let largest =
+        |rows: &[usize], key: usize| rows.iter().fold(0.0, |most: f64, row| most.larger_number(at(*row, key).abs()));
+    let effect = (0..keys.len()).map(|key| size(key) * largest(&around.concat(), key)).fold(scale, f64::larger);
+    // The derivative at the extreme number `place`. NaN if a small change of the key shifts the extreme to a neighbouring
+    // instant with another derivative.
     let extreme = |place: usize, key: usize| {
-        let (rows, own) = (&tied[place], at(found.rows[place], key));
-        let apart = largest(rows, &|row| at(row, key) - own);
-        let allowed = (AGREEMENT * largest(rows, &|row| at(row, key))).larger(ROUNDING * effect / weight(key));
-        if apart <= allowed { own } else { f64::NAN }
+        let (best, rows) = (found.rows[place], &around[place]);
+        let own = at(best, key);
+        let least = (AGREEMENT * largest(rows, key)).larger(ROUNDING * effect / size(key));
+        let has_kink = rows.iter().any(|row| {
+            let apart = (at(*row, key) - own).abs();
+            apart > least && (values[best] - values[*row]).abs() <= SMALL_CHANGE * size(key) * apart
+        });
+        if has_kink || is_kink(best) { f64::NAN } else { own }
     };
     let one = |key: usize| match (figure.statistic, found.rows.as_slice()) {
         (Statistic::MaxAbs, [row]) if values[*row] == 0.0 => f64::NAN,
         (Statistic::MaxAbs, [row]) => values[*row].signum() * extreme(0, key),
         (Statistic::Range, [_, _]) => extreme(0, key) - extreme(1, key),
         (Statistic::Max | Statistic::Min, [_]) => extreme(0, key),
+        (Statistic::At(_), [row]) if is_kink(*row) => f64::NAN,
         (Statistic::At(_), [row]) => at(*row, key),
         (Statistic::Rms, _) => {
             let squares: Vec<f64> = values.iter().map(|own| own * own).collect();

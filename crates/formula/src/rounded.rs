@@ -70,6 +70,12 @@ impl Rounded {
         self.value.is_nan()
     }
 
+    /// The number; NaN if it is undefined, or if nothing is known of it, for example after an overflow.
+    #[must_use]
+    pub fn known(self) -> f64 {
+        if self.error.is_finite() { self.value } else { f64::NAN }
+    }
+
     /// Whether the number is exactly zero.
     fn is_zero(self) -> bool {
         self.value == 0.0 && self.error == 0.0

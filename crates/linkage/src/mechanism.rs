@@ -345,7 +345,11 @@ impl Mechanism {
     }
 }
 
-fn check_masses(link: &Link) -> Result<()> {
+/// Checks mass and moment of inertia of a link.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for a negative or non-finite number, and for a moment of inertia without mass.
+pub fn check_masses(link: &Link) -> Result<()> {
     let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
     for (what, value) in [("mass", link.mass), (sentences::MOMENT_OF_INERTIA, link.inertia)] {
         if !(value >= 0.0 && value.is_finite()) {

@@ -17,7 +17,7 @@ use super::{keys, masses};
 use formula::{FormulaGraph, FormulaTree, Program, Rounded};
 use linkage::case::Case;
 use linkage::math::{Vec2, unit as direction};
-use linkage::mechanism::{Joint, Link, Mechanism};
+use linkage::mechanism::{Joint, Link, Mechanism, check_masses};
 
 /// Expressions of parameters, for keys with units. The expressions are evaluated together, and common parts only once.
 struct Expressions {
@@ -225,7 +225,7 @@ impl Renumbering {
         self.written(values, links, joints).is_some()
     }
 
-    /// Whether the crank of a case moves other links, and the masses and speeds are allowed.
+    /// Whether the crank of a case moves other links, and masses, moments of inertia and speeds are allowed.
     #[must_use]
     pub fn is_sound(case: &Case) -> bool {
         let mechanism: &Mechanism = &case.mechanism;
@@ -236,6 +236,7 @@ impl Renumbering {
         let is_crank = reaches.map(|place| (place - pivot).norm()).any(|length| length > 1e-9 * mechanism.size());
         is_crank
             && crank.points.iter().all(|point| point.local.iter().all(|part| part.is_finite()))
+            && mechanism.links().iter().all(|link| check_masses(link).is_ok())
             && masses::check(mechanism, &case.drives).is_ok()
             && masses::check_speeds(mechanism, &case.drives).is_ok()
     }

@@ -261,8 +261,7 @@ pub fn sampled_values(claim: &Claim, run: &Trajectory) -> Result<Vec<f64>> {
     let mut values = Vec::with_capacity(run.times().len());
     for row in 0..run.times().len() {
         let inputs: Vec<Rounded> = columns.iter().map(|column| Rounded::exact(column[row])).collect();
-        let found = program.run(&inputs)[0];
-        values.push(if found.is_undefined() { f64::NAN } else { found.value });
+        values.push(program.run(&inputs)[0].known());
     }
     Ok(values)
 }

@@ -96,6 +96,9 @@ impl SweepAxis {
             _ => return Err(wrong(sentences::no_spread(&spread))),
         };
         match spread {
+            Spread::Steps { from, to, .. } | Spread::Uniform { from, to } if !(to - from).is_finite() => {
+                Err(wrong(sentences::the_range_is_too_wide(&format_args!("{from:e}"), &format_args!("{to:e}"))))
+            }
             Spread::Normal { deviation, .. } | Spread::TruncatedNormal { deviation, .. } if !(deviation > 0.0) => {
                 Err(wrong(sentences::the_deviation_is_not_positive(&deviation)))
             }

@@ -106,8 +106,7 @@ impl FastCases {
                             let Tally::Column(column) = &self.tallies[*at].tally else { return false };
                             self.inputs.push(Rounded::exact(column[row]));
                         }
-                        let own = program.run(&self.inputs)[0];
-                        self.values.push(if own.is_undefined() { f64::NAN } else { own.value });
+                        self.values.push(program.run(&self.inputs)[0].known());
                     }
                     let Ok(sampled) = figure.on(&self.grid, &self.values) else { return false };
                     if *is_place { input(sampled.rows[0]) } else { sampled.value }

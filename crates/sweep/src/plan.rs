@@ -77,7 +77,7 @@ impl SweepPlan {
         prove_every: Option<u64>,
         part: Option<u64>,
     ) -> Result<SweepPlan> {
-        let scenario = assembled(&design, |values| {
+        let scenario = member(&design, |values| {
             let set = set.iter().cloned().chain(values).collect();
             Scenario::parse_as(&text, path, &StartRequest { set, ..StartRequest::default() })
         })?;
@@ -198,7 +198,7 @@ impl SweepPlan {
     /// The errors of [`SweepPlan::family`].
     pub fn solver(&self) -> Result<CaseSolver<'_>> {
         let family = self.family()?;
-        let member = assembled(&self.design, |values| family.member(&values)).ok();
+        let member = member(&self.design, |values| family.member(&values)).ok();
         let fast = member.and_then(|member| FastCases::of(self.design.axes(), &self.figures, &family, &member));
         Ok(CaseSolver { plan: self, family, fast })
     }
@@ -258,20 +258,16 @@ fn usual_part(cases: u64) -> u64 {
     (cases / 64).clamp(64, (cases / 10_000).clamp(20_000, 1_000_000))
 }
 
-/// Largest number of cases that are tried if the numbers of the file cannot be assembled.
+/// Largest number of cases that are tried if the numbers of the file are refused.
 const TRIED: u64 = 1000;
 
-/// A scenario of a sweep. The scenario has the numbers of the file. If these cannot be assembled, it has the numbers of
-/// the first case that can.
-fn assembled(design: &SweepDesign, scenario: impl Fn(Vec<(String, f64)>) -> Result<Scenario>) -> Result<Scenario> {
-    let of_file = scenario(Vec::new());
-    match of_file {
-        Err(error) if error.kind() == ErrorKind::Geometry => {
-            let mut cases = (0..design.cases().min(TRIED)).map(|case| scenario(design.setting_of(case)));
-            cases.find_map(Result::ok).ok_or(error)
-        }
-        of_file => of_file,
-    }
+/// A scenario of a sweep. The scenario has the numbers of the file. If these are refused, it has the numbers of the first
+/// case that is not.
+fn member(design: &SweepDesign, scenario: impl Fn(Vec<(String, f64)>) -> Result<Scenario>) -> Result<Scenario> {
+    scenario(Vec::new()).or_else(|error| {
+        let mut cases = (0..design.cases().min(TRIED)).map(|case| scenario(design.setting_of(case)));
+        cases.find_map(Result::ok).ok_or(error)
+    })
 }
 
 /// A message on one line.

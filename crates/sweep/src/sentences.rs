@@ -9,6 +9,7 @@ linkage::sentences! {
     no_spread(text) = "`{text}` is neither a grid nor a distribution";
     a_grid_has_a_whole_number(count) = "the number of values of a grid must be a whole number from 1 to 1e15; found {count}";
     the_deviation_is_not_positive(deviation) = "the standard deviation must be positive; found {deviation}";
+    the_range_is_too_wide(from, to) = "the range from {from} to {to} is too wide";
     the_limits_are_not_in_order(from, to) = "the lower limit must be less than the upper limit; found {from} and {to}";
     nothing_lies_between(from, to) = "the normal distribution has practically no values between {from} and {to}";
     // design.rs

@@ -54,14 +54,18 @@ pub struct Sensitivity {
     pub by_input: bool,
 }
 
+/// Relative derivative above which a figure is the rounding error of zero.
+const MOST_RELATIVE: f64 = 1e9;
+
 impl FigureSlopes {
     /// Relative derivative by the key with this index: the change of the figure in per cent if the key grows by one per
     /// cent.
-    /// `None` if the figure or the key is zero.
+    /// `None` if the key is zero, or the figure is zero or a rounding error of zero.
     #[must_use]
     pub fn relative(&self, keys: &[CaseKey], index: usize) -> Option<f64> {
         let (value, key) = (self.sampled.value, keys[index].value);
-        (value != 0.0 && key != 0.0).then(|| self.by[index] * key / value)
+        let relative = self.by[index] * key / value;
+        (value != 0.0 && key != 0.0 && !(relative.abs() > MOST_RELATIVE)).then_some(relative)
     }
 
     /// Indices of the keys, by decreasing magnitude of the relative derivative.

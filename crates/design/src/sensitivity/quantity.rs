@@ -57,7 +57,7 @@ impl Quantity {
         let all: Vec<Dual<f64, N>> = self.names.iter().map(named).collect();
         let inputs: Vec<Rounded> = all.iter().map(|own| Rounded::exact(own.value)).collect();
         let found = self.program.run(&inputs);
-        let mut sum = Dual::constant(found[0].value);
+        let mut sum = Dual::constant(found[0].known());
         for (own, partial) in all.iter().zip(&found[1..]) {
             for (slope, by) in sum.slopes.iter_mut().zip(&own.slopes) {
                 *slope += partial.value * by;

@@ -47,17 +47,13 @@ fn rival_of(values: &[f64], run: &Trajectory, case: &Case) -> Option<usize> {
     found.map(|place| order[place])
 }
 
-/// Largest difference between two values, divided by the largest value, at which only rounding distinguishes them.
-const TIED: f64 = 1e-12;
-
-/// The successive instants with the value of the extreme in the row `row`, at least three. Only the row itself if there
-/// are fewer.
-pub(super) fn plateau(row: usize, values: &[f64], run: &Trajectory) -> Vec<usize> {
+/// The successive instants around the row `row` whose values equal the value in this row, to 1e-6 of the largest value or
+/// to `rounding`.
+pub(super) fn plateau(row: usize, values: &[f64], run: &Trajectory, rounding: f64) -> Vec<usize> {
     let order = ascending(run.times());
     let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
-    let is_tied = |at: &&usize| (values[**at] - values[row]).abs() <= TIED * scale;
+    let allowed = (EQUAL * scale).larger(rounding);
+    let is_tied = |at: &&usize| (values[**at] - values[row]).abs() <= allowed;
     let (before, after) = order.split_at(order.iter().position(|own| *own == row).unwrap_or(0));
-    let tied: Vec<usize> =
-        before.iter().rev().take_while(is_tied).chain(after.iter().take_while(is_tied)).copied().collect();
-    if tied.len() < 3 { vec![row] } else { tied }
+    before.iter().rev().take_while(is_tied).chain(after.iter().take_while(is_tied)).copied().collect()
 }

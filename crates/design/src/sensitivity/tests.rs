@@ -167,6 +167,20 @@ fn kinks_are_told() {
         "{:?}",
         found.figures[2]
     );
+    // The slide moves along y, so that x is zero up to rounding at all instants, until the guide is inclined.
+    let tangent = of_repository("tangent");
+    let asked = SensitivityQuestion { keys: vec!["joints.bed.axis_deg".into()], ..question(&["range:link.block.x_m"]) };
+    let found = sensitivity(&tangent, &asked).unwrap();
+    assert!(
+        found.figures[0].has_kink && found.figures[0].relative(&found.keys, 0).is_none_or(f64::is_nan),
+        "{found:?}"
+    );
+    // The acceleration of the yoke is zero up to rounding at 90 deg.
+    let yoke = of_repository("scotch_yoke");
+    let keys = vec!["links.crank.points.O.y_mm".into()];
+    let asked = SensitivityQuestion { keys, ..question(&["at=90:link.yoke.a_m_s2", "at=60:link.yoke.a_m_s2"]) };
+    let found = sensitivity(&yoke, &asked).unwrap();
+    assert_eq!([0, 1].map(|index| found.figures[index].has_kink), [true, false], "{found:?}");
     // The square of a sine has two equal maxima per turn.
     let found = sensitivity(&scenario, &question(&["max:sin(link.crank.angle_rad)^2", "max:point.A.y_m"])).unwrap();
     assert!(found.figures[0].rival.is_some(), "{:?}", found.figures[0]);
