@@ -18,7 +18,7 @@ mod tolerance;
 use crate::sentences;
 use std::collections::BTreeMap;
 
-use formula::NodeShape;
+use formula::{Function, NodeShape};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -68,8 +68,11 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
             | Statistic::Mean
             | Statistic::Rms => found.rows.iter().map(|row| plateau(*row, &values, &run, ROUNDING)).collect(),
         };
-        let is_magnitude = matches!(&claim.channels[..], [(_, own)] if own.magnitude)
-            && matches!(claim.tree.shape, NodeShape::Name(_));
+        let is_magnitude = match &claim.tree.shape {
+            NodeShape::Name(name) => claim.channels.iter().any(|(own, printed)| own == name && printed.magnitude),
+            NodeShape::Call(function, _) => matches!(function, Function::Abs | Function::Sqrt),
+            NodeShape::Number(_) | NodeShape::Negative(_) | NodeShape::Pair(..) => false,
+        };
         sampled.push(Sampled { found, around, values, is_magnitude });
     }
     let rows = rows(&sampled, case.grid.len());
@@ -153,7 +156,7 @@ struct Sampled {
     /// For each row of `found`: the successive instants with nearly the same value.
     around: Vec<Vec<usize>>,
     values: Vec<f64>,
-    /// Whether the quantity is the magnitude of a vector.
+    /// Whether the quantity is an absolute value, the magnitude of a vector, or another square root.
     is_magnitude: bool,
 }
 
@@ -176,7 +179,7 @@ const AGREEMENT: f64 = 1e-6;
 /// have such values.
 const ROUNDING: f64 = 1e-9;
 
-/// Largest magnitude of a vector that counts as zero, divided by the largest magnitude.
+/// Largest value of a magnitude or square root that counts as zero, divided by the largest value.
 const ZERO: f64 = 1e-12;
 
 /// Change of a key, divided by its value, that counts as small. A change that is a thousand times smaller than any
