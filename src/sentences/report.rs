@@ -423,7 +423,9 @@ found down to: every fault larger than this size is found in every scenario. The
     figure_over_all_instants(figure, value) = "{figure} = {value}, over all instants";
     figure_at_instants(figure, value, instants) = "{figure} = {value} at {instants}";
     another_extreme_is_as_large(instant) = "kink: the figure has the same extreme again at {instant}; the derivatives hold only for changes that leave the extreme at the first instant";
-    THE_FIGURE_HAS_A_KINK = "kink: the figure is the absolute value of zero, the magnitude of a zero vector, or an extreme that several successive instants share";
+    THE_FIGURE_HAS_A_KINK =
+        "kink: the figure is the absolute value of zero, the magnitude of a zero vector, or an extreme that several \
+         successive instants share";
     further_keys(count) = "{count} further keys: a table (.csv) contains all";
     INSTANTS_KEEP_THEIR_INPUTS = "derivatives at constant inputs of the instants";
     INSTANTS_KEEP_THEIR_TIMES = "derivatives at constant times of the instants";

@@ -8,7 +8,8 @@ linkage::sentences! {
     write_min_or_max_of(figures) = "write `min:` or `max:` and one of {figures}";
     // report/sweep.rs
     a_shard_is_stored(number, count, directory, done, refused, stored) =
-        "shard {number} of {count} is stored in {directory}: {done}, {refused} of them refused; stored before: {stored}";
+        "shard {number} of {count} is stored in {directory}: {done}, {refused} of them refused; stored before: \
+         {stored}";
     cases_are_in(table, cases, solved) = "{table}: {cases}, {solved} solved";
     cases_refused(refused) = "{refused} refused; each reason has the numbers of its first case:";
     and_further_reasons(further) = "and {further}";

@@ -145,8 +145,8 @@ fn impossible_cases_are_refused_with_their_reasons() {
     assert!(text(&rows[1], "reason").contains("cannot be assembled"), "{rows:?}");
 }
 
-/// A rocker with a moment of inertia but no mass is refused in a batch as it is by `solve`. A number that is too large for
-/// a double is not taken for zero. The width of a range must be a number.
+/// A rocker with a moment of inertia but no mass is refused in a batch as it is by `solve`.
+/// A number that is too large for a double is not taken for zero. The width of a range must be a number.
 #[test]
 fn regress_impossible_numbers_are_refused() {
     let place = Place::empty();

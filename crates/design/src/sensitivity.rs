@@ -59,21 +59,16 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
     for (figure, claim) in question.figures.iter().zip(&claims) {
         let values = scenario::sampled_values(claim, &run)?;
         let found = figure.of(&run, &values)?;
-        let around = match figure.statistic {
-            Statistic::At(_) => found.rows.iter().map(|row| vec![*row]).collect(),
-            Statistic::Max
-            | Statistic::Min
-            | Statistic::MaxAbs
-            | Statistic::Range
-            | Statistic::Mean
-            | Statistic::Rms => found.rows.iter().map(|row| plateau(*row, &values, &run, ROUNDING)).collect(),
-        };
+        let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
+        let is_at = matches!(figure.statistic, Statistic::At(_));
+        let around = |row: &usize| if is_at { vec![*row] } else { plateau(*row, &values, &run, scale, ROUNDING) };
+        let around = found.rows.iter().map(around).collect();
         let is_magnitude = match &claim.tree.shape {
             NodeShape::Name(name) => claim.channels.iter().any(|(own, printed)| own == name && printed.magnitude),
             NodeShape::Call(function, _) => matches!(function, Function::Abs | Function::Sqrt),
             NodeShape::Number(_) | NodeShape::Negative(_) | NodeShape::Pair(..) => false,
         };
-        sampled.push(Sampled { found, around, values, is_magnitude });
+        sampled.push(Sampled { found, around, values, scale, is_magnitude });
     }
     let rows = rows(&sampled, case.grid.len());
     let derived = derived(case, slopes, &chosen, &claims, &rows, by_input)?;
@@ -81,15 +76,15 @@ pub fn sensitivity_by(scenario: &Scenario, slopes: &CaseSlopes, question: &Sensi
     let mut figures = Vec::with_capacity(sampled.len());
     for (index, own) in sampled.into_iter().enumerate() {
         let figure = &question.figures[index];
-        check_agreement(figure, &own.found, &own.values, index, &derived)?;
+        check_agreement(figure, &own, index, &derived)?;
         let by = figure_slopes(figure, &own, index, &derived, &keys);
-        let Sampled { found, values, .. } = own;
+        let Sampled { found, values, scale, .. } = own;
         let has_kink = by.iter().any(|own| own.is_nan());
         figures.push(FigureSlopes {
             figure: figure.clone(),
             unit: claims[index].unit().into(),
             instants: found.rows.iter().map(|row| run.told(*row).to_string()).collect(),
-            rival: rival(figure.statistic, &values, &run, case).map(|row| run.told(row).to_string()),
+            rival: rival(figure.statistic, &values, &run, case, scale).map(|row| run.told(row).to_string()),
             sampled: found,
             by,
             has_kink,
@@ -156,6 +151,8 @@ struct Sampled {
     /// For each row of `found`: the successive instants with nearly the same value.
     around: Vec<Vec<usize>>,
     values: Vec<f64>,
+    /// The largest absolute value.
+    scale: f64,
     /// Whether the quantity is an absolute value, the magnitude of a vector, or another square root.
     is_magnitude: bool,
 }
@@ -182,20 +179,13 @@ const ROUNDING: f64 = 1e-9;
 /// Largest value of a magnitude or square root that counts as zero, divided by the largest value.
 const ZERO: f64 = 1e-12;
 
-/// Change of a key, divided by its value, that counts as small. A change that is a thousand times smaller than any
-/// tolerance must not shift an extreme.
+/// Change of a key, divided by its value, that counts as small. Tolerances are larger.
 const SMALL_CHANGE: f64 = 1e-9;
 
 /// Checks that the solution in dual numbers has the values of side 1.
 /// If the values differed, the derivatives would belong to another mechanism.
-fn check_agreement(
-    figure: &TurnFigure,
-    found: &SampledFigure,
-    values: &[f64],
-    index: usize,
-    derived: &Derived,
-) -> Result<()> {
-    let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
+fn check_agreement(figure: &TurnFigure, sampled: &Sampled, index: usize, derived: &Derived) -> Result<()> {
+    let Sampled { found, values, scale, .. } = sampled;
     let allowed = (AGREEMENT * scale).larger(ROUNDING);
     for &row in &found.rows {
         let own = derived.at(index, row).value;
@@ -215,17 +205,16 @@ fn figure_slopes(
     derived: &Derived,
     keys: &[CaseKey],
 ) -> Vec<f64> {
-    let Sampled { found, around, values, is_magnitude } = sampled;
-    let scale = values.iter().fold(0.0, |most: f64, own| most.larger(own.abs()));
+    let Sampled { found, around, values, scale, is_magnitude } = sampled;
     let at = |row: usize, key: usize| derived.at(index, row).slopes[key];
     let is_kink = |row: usize| *is_magnitude && values[row] <= ZERO * scale;
     // The size of a key; one unit if its value is zero.
     let size = |key: usize| if keys[key].value == 0.0 { 1.0 } else { keys[key].value.abs() };
     let largest =
         |rows: &[usize], key: usize| rows.iter().fold(0.0, |most: f64, row| most.larger_number(at(*row, key).abs()));
-    let effect = (0..keys.len()).map(|key| size(key) * largest(&around.concat(), key)).fold(scale, f64::larger);
-    // The derivative at the extreme number `place`. NaN if a small change of the key shifts the extreme to a neighbouring
-    // instant with another derivative.
+    let effect = (0..keys.len()).map(|key| size(key) * largest(&around.concat(), key)).fold(*scale, f64::larger);
+    // The derivative at the extreme number `place`.
+    // NaN if a small change of the key shifts the extreme to a neighbouring instant with another derivative.
     let extreme = |place: usize, key: usize| {
         let (best, rows) = (found.rows[place], &around[place]);
         let own = at(best, key);

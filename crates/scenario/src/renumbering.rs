@@ -38,14 +38,11 @@ impl Expressions {
             let mut meaning = |name| {
                 let place = parameters.place(name)?;
                 let input = (place, parameters.list()[place].conversion(name, wanted));
-                let known = names.iter().position(|own| *own == input);
-                Some((
-                    name,
-                    known.unwrap_or_else(|| {
-                        names.push(input);
-                        names.len() - 1
-                    }),
-                ))
+                let at = names.iter().position(|own| *own == input).unwrap_or(names.len());
+                if at == names.len() {
+                    names.push(input);
+                }
+                Some((name, at))
             };
             let words = tree.names().into_iter().map(|(name, _)| name).filter(|name| *name != "pi");
             meanings.push(words.map(&mut meaning).collect::<Option<Vec<_>>>()?);
@@ -71,7 +68,6 @@ impl Expressions {
 }
 
 /// Where a number comes from, in the unit of its key.
-#[derive(Clone, Copy)]
 enum Origin {
     /// The varied number with this index.
     Varied(usize),

@@ -261,8 +261,8 @@ fn usual_part(cases: u64) -> u64 {
 /// Largest number of cases that are tried if the numbers of the file are refused.
 const TRIED: u64 = 1000;
 
-/// A scenario of a sweep. The scenario has the numbers of the file. If these are refused, it has the numbers of the first
-/// case that is not.
+/// A scenario of a sweep. The scenario has the numbers of the file.
+/// If these are refused, it has the numbers of the first case that is not.
 fn member(design: &SweepDesign, scenario: impl Fn(Vec<(String, f64)>) -> Result<Scenario>) -> Result<Scenario> {
     scenario(Vec::new()).or_else(|error| {
         let mut cases = (0..design.cases().min(TRIED)).map(|case| scenario(design.setting_of(case)));

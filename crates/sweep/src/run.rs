@@ -76,7 +76,8 @@ impl SweepTally {
 /// After every part, `progress` is called with the numbers of finished cases.
 /// If `progress` returns `Break`, the sweep stops.
 /// If the proof of a case disagrees, the sweep stops after the part of this case; finished parts remain stored.
-/// If the proof of a stored case disagrees, no further case is solved. If the table is joined already, no case is solved.
+/// If the proof of a stored case disagrees, no further case is solved.
+/// If the table is joined already, no case is solved.
 /// Without `shard`, the parts are joined to one table while further parts are solved.
 /// The summary is that of [`SweepSummary::of`] with the goal `goal`. It is `None` unless this call has solved all cases
 /// and joined them.

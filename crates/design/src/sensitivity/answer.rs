@@ -35,8 +35,9 @@ pub struct FigureSlopes {
     /// Value of the input at a second, equal extreme; `None` if there is only one extreme.
     /// With two equal extremes, the derivatives are valid only for changes that leave the extreme at the first instant.
     pub rival: Option<String>,
-    /// Whether the figure has a kink with respect to a key. The figure is then the absolute value of zero, the magnitude
-    /// of a zero vector, or an extreme that is reached at successive instants whose derivatives differ.
+    /// Whether the figure has a kink with respect to a key.
+    /// The figure is then the absolute value of zero, the magnitude of a zero vector, or an extreme that is reached at
+    /// successive instants whose derivatives differ.
     pub has_kink: bool,
 }
 

@@ -9,8 +9,8 @@ use pulp::Simd;
 /// Number of columns in the working memory for the known forces on a link.
 pub(super) const OF_LOAD: usize = 5;
 
-/// The resultant of the known forces on a link (2 columns), its moment about the link's pole (1), and the world position
-/// of this pole (2).
+/// The resultant of the known forces on a link (2 columns), its moment about the link's pole (1), and the world
+/// position of this pole (2).
 #[derive(Clone, Copy)]
 pub(super) struct LoadColumns<'a, S: Simd>(Columns<'a, S>);
 
