@@ -55,10 +55,13 @@ impl SweepStore {
                 return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_DIRECTORY));
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                // Another process may write the plan of the same sweep at this moment.
                 let entries = fs::read_dir(directory).into_iter().flatten().flatten();
                 let mut names = entries.map(|own| own.file_name().to_string_lossy().into_owned());
                 if let Some(name) = names.find(|name| !files::is_temporary(name)) {
+                    // Another process of the same sweep may have written the plan since the attempt to read it.
+                    if at.is_file() {
+                        return SweepStore::open(directory, plan);
+                    }
                     let message = sentences::holds_other_files(&directory.display(), &files::visible(&name));
                     return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_DIRECTORY));
                 }
